@@ -110,7 +110,7 @@ class LSystemError(Exception):
         """The line at fault with a caret under the place; a window of it where the line is long."""
         if self.source is None or self.line is None or self.column is None or self.end is None:
             return ""
-        line = self.source.split("\n")[self.line - 1]
+        line = self.source.split("\n")[self.line - 1].removesuffix("\r")
         first = max(0, self.column - 60)
         shown = "".join(map(printable, line[first : first + 100])).rstrip()
         carets = "^" * max(1, min(self.end - self.column, len(shown) - (self.column - 1 - first)))

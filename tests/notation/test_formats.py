@@ -838,6 +838,88 @@ def test_a_text_is_the_system_that_it_means(text: str, meant: str) -> None:
     assert (str(found), found.steps) == (str(wanted), wanted.steps)
 
 
+PLAIN_WAYS = {
+    "semicolons at the ends of lines": ("axiom: %s;\n%s;\nangle: %g;", "{} -> {}", ";\n"),
+    "commas at the ends of lines": ("axiom: %s,\n%s,\nangle: %g", "{} -> {}", ",\n"),
+    "quotation marks": ("Axiom: '%s'\n%s\nAngle: %g", "'{}' -> '{}'", "\n"),
+    "pictographs": ("🌱 Axiom: %s\n%s\n📐 Angle: %g°", "🌿 {} → {}", "\n"),
+    "assignments": ("axiom ← %s\n%s\nangle ← %g°", "{} ← {}", "\n"),
+    "roman numbers": ("(i) Start: %s\n%s\n(x) Angle: %g", "(iv) {} → {}", "\n"),
+    "a set": ("Axiome : ω = %s\nRègles : P = {%s}\nAngle : δ = %g°", "{} → {}", ", "),
+    "the word rule": ("Start: %s\n%s\nAngle: %g", "rule {} {}", "\n"),
+    "an angle for an arrow": ("Axiom: %s\nRules:\n%s\nAngle = %g", "{} > {}", "\n"),
+    "members in their order": ('["one", "%s", {%s}, %g, 1]', '"{}": "{}"', ", "),
+    "one line": ("One: %s; %s; %g", "{}={}", "; "),
+    "a derivation below": ("Axiom: %s\n%s\nAngle: %g\nDerivation: A ⇒ AB ⇒ ABA", "{} → {}", "\n"),
+}
+"""Ways to write a system: all of it, with its axiom, its rules and its angle; a rule; and what is between two rules."""
+
+
+@pytest.mark.parametrize(("whole", "rule", "between"), PLAIN_WAYS.values(), ids=PLAIN_WAYS)
+def test_a_system_of_the_catalogue_is_read_whatever_is_around_its_words(whole: str, rule: str, between: str) -> None:
+    for meant in (KOCH, PLANT, *(each for each in map(system, PLAIN) if "\\" not in str(each))):
+        rules = between.join(rule.format(each.predecessor.symbol, word(each.successor)) for each in meant.productions)
+        found = read(whole % (word(meant.axiom), rules, float(meant.angle)))
+        assert same(found, meant), found.notes
+
+
+def test_a_constant_of_a_sentence_is_one_where_a_value_has_its_name() -> None:
+    text = "Axiom: A(1), rule: A(s) → F(s)[+A(s/R)], {}, angle: 85°"
+    assert same(read(text.format("where R = 1.5")), read("R = 1.5\nangle: 85\naxiom: A(1)\nA(s) -> F(s)[+A(s/R)]"))
+    assert read(text.format("R = 1.5, S = 2")).constants == read("R = 1.5\naxiom: A").constants
+
+
+@pytest.mark.parametrize("condition", ["{s > 1}", "if s > 1", "when s > 1", ": s > 1"])
+def test_a_condition_is_one_however_it_is_set_apart(condition: str) -> None:
+    assert same(read(f"Start: A(3)\nA(s) {condition} → F(s)A(s-1)"), read("axiom: A(3)\nA(s) : s > 1 -> F(s)A(s-1)"))
+
+
+def test_the_end_of_a_line_of_windows_is_not_shown() -> None:
+    with pytest.raises(ModelSyntaxError) as found:
+        read("Axiom: F\r\nF ->\r\n")
+    assert "?" not in str(found.value)
+
+
+def test_a_condition_before_its_rule_is_refused_and_not_dropped() -> None:
+    with pytest.raises(ModelSyntaxError, match="before the condition") as found:
+        read("Start: A(3)\nif s > 1: A(s) → F(s)A(s-1)")
+    assert (found.value.line, found.value.column) == (2, 4)
+
+
+@pytest.mark.parametrize("second", ["and B with A", ", B by A", "and every B with A"])
+def test_a_sentence_that_replaces_two_symbols_has_two_rules(second: str) -> None:
+    assert same(read(f"Replace A with AB {second}. Start with A."), read("axiom: A\nA -> A B\nB -> A"))
+    with pytest.raises(LSystemError):
+        read(f"Start with A {second}.")
+
+
+def test_a_soft_hyphen_is_a_minus_only_where_a_text_has_none() -> None:
+    assert keyboard_signs("F→F[\u00adF] plants to be ma\u00adny\u00ad").text == "F→F[-F] plants to be many"
+    assert keyboard_signs("F→F\u00ad[-F]").text == "F→F[-F]"
+
+
+def test_a_parameter_called_n_is_no_number_of_steps() -> None:
+    printed = "n=300\nω : A(0)\np1 : A(n) : * → F(n)A(n+1)"
+    assert (read(printed).steps, read(printed).constants) == (300, ())
+    assert read("n=300\nω : A(0)\np1 : A(k) : * → F(n)A(k+1)").steps is None
+
+
+def test_an_angle_alone_below_a_printed_rule_is_the_angle_unless_one_is_given() -> None:
+    assert read("ω : F\np1 : F → F+F\n22.5°").angle == read("angle: 22.5\naxiom: F").angle
+    assert read("δ = 60°\nω : F\np1 : F → F+F\n22.5°").angle == 60
+
+
+def test_digits_that_fractint_passes_over_are_told() -> None:
+    assert any("passes over digits" in note for note in read("A { Angle 6\nAxiom F\nF=F2+F\n}").notes)
+    assert not any("digits" in note for note in read("A { Angle 6\nAxiom F2\nF=C2F\n2=F\n}").notes)
+
+
+@pytest.mark.parametrize("page", ["F; F=F+F; 60; 4; 5", "F; 60; 4", "A1; F=F+F; F+F; 60", "F; F=F+F" + "; 60" * 50])
+def test_a_line_with_other_members_is_no_list(page: str) -> None:
+    with contextlib.suppress(LSystemError):
+        assert "is read as the axiom" not in " ".join(read(page).notes)
+
+
 @pytest.mark.parametrize("name", ["A", "b"])
 @pytest.mark.parametrize(
     "page",
@@ -845,6 +927,7 @@ def test_a_text_is_the_system_that_it_means(text: str, meant: str) -> None:
         'all = [{"name": "A", "axiom": "A", "rules": {"A": "AA"}}, {"name": "b", "axiom": "b", "rules": {"b": "bb"}}]',
         "a) Start: A\nA => AA\n\nb) Start: b\nb => bb\n",
         '[A]\naxiom = "A"\n[A.rules]\nA = "AA"\n[b]\naxiom = "b"\n[b.rules]\nb = "bb"\n',
+        'all = {"A": ("A", {"A": "A+A"}, 60), "b": ("b", {"b": "b+b"}, 4, 90), "c": ("b", {"b": "b"}, 1, 2, 3)}',
     ],
 )
 def test_each_of_several_systems_has_its_name(page: str, name: str) -> None:

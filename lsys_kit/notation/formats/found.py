@@ -212,10 +212,14 @@ def _sign(text: str, values: str | None, signs: Mapping[str, str]) -> tuple[str,
     return made.removesuffix(" !").replace("{x}", values or ""), "{x}" in made or made.endswith(" !")
 
 
+CONDITION = re.compile(r":|\{|(?<=[ \t)])(?:if|when)(?=[ \t])")
+"""How the condition of a rule begins."""
+
+
 def _head(passage: Passage, found: Found) -> Iterator[Edit]:
     """What stands before the arrow: words on both sides of "<" and ">", and a condition as it stands."""
-    colon = passage.text.find(":")
-    end = len(passage.text) if colon < 0 else colon
+    condition = CONDITION.search(passage.text)
+    end = condition.start() if condition else len(passage.text)
     depth, at = 0, 0
     for index, sign in enumerate(passage.text[:end] + "\0"):
         depth += (sign == "(") - (sign == ")")
@@ -226,8 +230,9 @@ def _head(passage: Passage, found: Found) -> Iterator[Edit]:
             if sign != "\0":
                 yield passage.piece(index, index + 1, f" {sign} ")
             at = index + 1
-    if colon >= 0:
-        yield passage.piece(colon, len(passage.text), f" {_condition(passage.text[colon:])}")
+    if condition:
+        said = passage.text[condition.end() :].removesuffix("}")
+        yield passage.piece(end, len(passage.text), f" :{_condition(said)}")
 
 
 def _condition(text: str) -> str:
@@ -261,7 +266,7 @@ def number_text(value: Fraction) -> str:
 
 def _digits(found: Found) -> list[str]:
     """The digits that are symbols."""
-    heads = (Passage(re.split(":", rule.head.text)[0], 0) for rule in found.rules)
+    heads = (Passage(CONDITION.split(rule.head.text)[0], 0) for rule in found.rules)
     words = [*(found.axiom or ()), *heads, *(part for rule in found.rules for part in rule.tail)]
     seen = {word.text[a:b] for word in words for a, b, values in symbols_in(word.text, found.names) if not values}
     return sorted({*filter(str.isdigit, seen), *(symbol for symbol in found.drawn if symbol.isdigit())})
@@ -369,7 +374,8 @@ def completed(found: Found) -> Found:
         return found
     head = found.rules[0].head
     symbol = next((head.part(start, end) for start, end, values in symbols_in(head.text, found.names) if not values), None)
-    if symbol is None or not symbol.text.isalnum():
+    again = symbol and (len(symbol.text) == 1 or symbol.text in "".join(part.text for part in found.rules[0].tail))
+    if symbol is None or not symbol.text.isalnum() or not again:
         return found
     return replace(
         found,
@@ -407,12 +413,13 @@ def chance_of(text: str | None) -> Fraction | None:
 
 _PI = r"(?:[A-Za-z]++\.|M_)?(?:pi|π)"
 _N = r"(-?\d++(?:[.,]\d++)?)"
-_ANGLES: Sequence[tuple[re.Pattern[str], Callable[[Fraction], Fraction]]] = (
+_ANGLES: Sequence[tuple[re.Pattern[str], Callable[..., Fraction]]] = (
     (re.compile(rf"\A(?:[A-Za-z]++\.)?(?:to_?)?(?:radians|deg2rad)\s*\(\s*{_N}\s*\)", re.IGNORECASE), lambda n: n),
     (re.compile(rf"\A{_N}\s*\*\s*+\(?\s*{_PI}\s*/\s*180(?:\.0*)?\s*+\)?", re.IGNORECASE), lambda n: n),
     (re.compile(rf"\A{_PI}\s*/\s*180(?:\.0*)?\s*\*\s*{_N}", re.IGNORECASE), lambda n: n),
     (re.compile(rf"\A{_PI}\s*/\s*{_N}", re.IGNORECASE), lambda n: 180 / n),
     (re.compile(rf"\A{_N}\s*+\*?\s*{_PI}", re.IGNORECASE), lambda n: 180 * n),
+    (re.compile(rf"\A{_N}\s*+\*?\s*{_PI}\s*/\s*{_N}", re.IGNORECASE), lambda n, parts: 180 * n / parts),
     (re.compile(r"\A1/(\d++)[ ](?:of an?[ ])?(?:full[ ])?(?:turn|circle|revolution)"), lambda n: 360 / n),
     (re.compile(rf"\A360\.?0*°?\s*/\s*{_N}°?"), lambda n: 360 / n),
 )
@@ -429,8 +436,8 @@ def angle_of(text: str) -> Fraction | None:
     text = text.strip().lstrip("±").rstrip(".;")[:60]
     for pattern, degrees in _ANGLES:
         match = pattern.fullmatch(text)
-        if match and (number := Fraction(match[1].replace(",", "."))):
-            return degrees(number)
+        if match and all(numbers := [Fraction(each.replace(",", ".")) for each in match.groups()]):
+            return degrees(*numbers)
     written = _NUMBER.fullmatch(text)
     if written is None:
         return None

@@ -6,7 +6,7 @@ import re
 from collections.abc import Sequence
 
 from lsys_kit.notation.formats.found import Passage, tables, unquoted
-from lsys_kit.notation.formats.parts import ANY_ARROW, ARROW, fields
+from lsys_kit.notation.formats.parts import ANY_ARROW, ARROW, fields, is_word
 from lsys_kit.notation.syntax.text.transcript import Edit, Transcript, assembled, edited
 
 _LATEX = re.compile(r"\\(?:begin|end|omega|delta|rightarrow|mapsto|to|theta|circ|text|quad)\b")
@@ -14,7 +14,8 @@ _MACROS = {
     "omega": "ω", "delta": "δ", "theta": "θ", "quad": "  ", "qquad": "  ", "circ": "°", "ldots": "", "left": "", "right": "",
     "item": "", "centering": "", "hfill": "  ",
     "to": "→", "rightarrow": "→", "Rightarrow": "→", "longmapsto": "→",
-    "longrightarrow": "→", "mapsto": "→", "varepsilon": "ε", "epsilon": "ε", "lbrace": "{", "rbrace": "}",
+    "longrightarrow": "→", "gets": "←", "leftarrow": "←",
+    "mapsto": "→", "varepsilon": "ε", "epsilon": "ε", "lbrace": "{", "rbrace": "}",
 }  # fmt: skip
 _MACRO = re.compile(
     r"\\(?:begin|end)\{[^{}\n]*\}(?:\{[^{}\n]*\})?|\^?\{?\\circ\}?"
@@ -42,10 +43,12 @@ _BROKEN_DELTA = re.compile(r"(?<=,[ ])[68](?=[ ]?=[ ]?\d{1,3}(?:\.\d+)?[ ]?°)")
 """What the recognition of characters makes of an arrow, and of a δ."""
 _MARKS = re.compile(
     r"^[ \t]*```.*$|\*\*|`|\b__(?=\w)|(?<=\w)__(?!\w)|^(?=[^\n|]*\|)[ \t|:-]++$"
-    r"|^#+[ ](?![ ]*+(?:define|ignore|include)\b)|^(?:[ ]?>){1,4}[ ]"
+    r"|^#+[ ](?![ ]*+(?:define|ignore|include)\b)|^(?:[ ]?>){1,4}[ ](?![:=])"
     r"|^\[?\d{1,2}:\d{2}(?::\d{2})?\]?[ ]<[^<>\n]{1,30}>[ ]|^[:;*#]{1,4}[ ]?(?=''')",
     re.MULTILINE,
 )
+_ASSIGNED = re.compile(r"^[ \t]*+\w++[ \t]*+(←)", re.MULTILINE)
+"""An assignment, as algorithms are printed."""
 _MARKDOWN = re.compile(
     r"^(?:[ \t]*+(?:[-*+•]|\d{1,2}[.)])[ \t]++(?:[^`\n]*`){2}"
     r"|[ \t]*+(?:[-*+•][ \t]++)?(?:\*\*|__)[A-Za-z][^*_=(\n]{0,40}(?:\*\*|__))",
@@ -58,7 +61,7 @@ _DOLLARS = re.compile(r"\$(?=[^\s$])([^$\n]*[^\s$\\])\$(?!\w)")
 
 
 _ESCAPED_TURN, _BARE_TURN = re.compile(r"\\[-+]"), re.compile(r"(?<!\\)(?:\+|-(?![->]))|/|&")
-_ESCAPE = re.compile(r"\\(?=[-+\[\]*_|])")
+_ESCAPE = re.compile(r"\\(?=[-+\[\]*_|<>])")
 """What Markdown has before signs that are no marks; where none is without it, it is no roll."""
 
 
@@ -100,11 +103,43 @@ def page_text(before: Transcript) -> Transcript:
     if fonts or _LATEX.search(text):
         before = edited(before, (Edit(*match.span(), _macro(match)) for match in _MACRO.finditer(text)))
     edits = [Edit(*match.span(), "") for match in _MARKS.finditer(before.text)]
+    edits += [Edit(*match.span(1), ":=") for match in _ASSIGNED.finditer(before.text)]
     edits += [Edit(*match.span(), match[1]) for match in _STRONG.finditer(before.text)]
     edits += [Edit(*match.span(), f"\n{match[1]}\n") for match in _RULE_OF_TIKZ.finditer(before.text)]
     for match in _DOLLARS.finditer(before.text):
         edits += [Edit(match.start(), match.start() + 1, ""), Edit(match.end() - 1, match.end(), "")]
-    return without_columns(_without_tables(edited(before, edits) if edits else before, keyed))
+    return _as_lines(without_columns(_without_tables(edited(before, edits) if edits else before, keyed)))
+
+
+_NUMBER, _RULE, _NAME = (
+    re.compile(rf"[ ]*+{each}") for each in (r"\d++(?:\.\d++)?[ ]*+°?[ ]*+", rf"\w[ ]*+(?:{ARROW}|=)", r"\w[\w ]*+:[ ]")
+)
+_MOST_FIELDS = 40
+_IN_ORDER = ("start", "angle", "steps"), ("axiom", "angle", "number of steps")
+"""What a word and numbers are, without names: as it is typed, and as it is said."""
+
+
+def _as_lines(before: Transcript) -> Transcript:
+    """A text that is one line of a word, rules and numbers with semicolons between them, as a list of named parts."""
+    text = before.text.rstrip("; \n")
+    if "\n" in text or not 1 < text.count(";") < _MOST_FIELDS:
+        return before
+    name = _NAME.match(text)
+    parts = [Passage(each[0], each.start()) for each in re.finditer(r"[^;]+", text)]
+    fields = [each.part(name.end() if name and not each.at else 0) for each in parts]
+    numbers = [each for each in fields if _NUMBER.fullmatch(each.text)]
+    rules = [each for each in fields if _RULE.match(each.text)]
+    words = [each for each in fields if each not in (*numbers, *rules)]
+    if len(words) != 1 or not is_word(words[0].text) or len(numbers) > 2:
+        return before
+    called = dict(zip((*words, *numbers), zip(*_IN_ORDER, strict=True), strict=False))
+    typed = ((each, f"{called[each][0]}: " if each in called else "") for each in fields)
+    pieces = (
+        (Edit(each.at, each.at, name), each.piece(0, len(each.text), each.text), Edit(each.at, each.at, "\n"))
+        for each, name in typed
+    )
+    notes = [f'"{each.text}" is read as the {kind}.' for each, (_, kind) in called.items()]
+    return assembled(before, [edit for three in pieces for edit in three], notes)
 
 
 def is_markdown(text: str) -> bool:

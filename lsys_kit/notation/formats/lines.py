@@ -13,6 +13,7 @@ from itertools import groupby, pairwise
 
 from lsys_kit.errors import ModelSyntaxError, quotable
 from lsys_kit.notation.formats.found import (
+    CONDITION,
     Found,
     Passage,
     Rule,
@@ -33,6 +34,7 @@ from lsys_kit.notation.formats.parts import (
     BEFORE,
     BLANKS,
     COMMENT,
+    DERIVATION,
     NOTHING,
     Part,
     end_of_value,
@@ -66,7 +68,8 @@ _REFERENCE = re.compile(r"\s*(?:\[\d{1,3}\]|\(\d{1,3}\)|\d{2,4}|[-–][ ]?\d{1,4
 _WITH_CHANCE = re.compile(r"(\w)[ \t]*(\((?:0?\.\d+|\d{1,3}(?:\.\d+)?[ \t]?%|\d{1,3}/[1-9]\d{0,2})\))")
 """What is replaced, with its probability in brackets."""
 _MARKED = re.compile(
-    r"&(?:\w{2,8}|#\d{1,6});|<(?:b|br|p|tt|td)\b[^<>\n]{0,99}>|\*\*|`|\\begin\{|\\displaystyle|\\(?:text|math)tt\b|\\verb\b"
+    r"&(?:\w{2,8}|#\d{1,6});|^[ \t]*+(?:[☀-➓🌀-🫿]|\([ivx]{1,4}\)[ \t])|\\-\\?>"
+    r"|<(?:b|br|p|tt|td)\b[^<>\n]{0,99}>|\*\*|`|\\begin\{|\\displaystyle|\\(?:text|math)tt\b|\\verb\b"
     r"|\{\\tt\b|^[ \t]*+set[ ]\[|^[ ]*+(?:axiom|start|angle)\t"
     r"|^[ \t]*+\|?[ \t]*+:?-{3,}+:?[ \t]*+\||^[ \t]*+\|[ ][^|\n]++(?<=[ ])\|[ ][^\n]*\|[ \t]*+$",
     re.IGNORECASE | re.MULTILINE,
@@ -88,7 +91,8 @@ def _is_foreign(item: Part, text: str) -> bool:
     if item.kind and COMMENT.search(text, item.start, item.end):
         return True
     if item.kind in ("", "above"):
-        return (_SENTENCE.search(text, item.start, item.end) or _REFERENCE.fullmatch(text, item.start, item.end)) is not None
+        others = (_SENTENCE.search, _REFERENCE.fullmatch, DERIVATION.search)
+        return any(other(text, item.start, item.end) for other in others)
     if item.kind == "rule" and item.match:
         labelled = item.match["label"] and not re.match(r"[pP]_?\d", item.match["label"])
         return _OWN_ARROW.fullmatch(item.match["arrow"]) is None or bool(
@@ -96,6 +100,8 @@ def _is_foreign(item: Part, text: str) -> bool:
             or item.match["first"]
             or item.match["within"]
             or _WITH_CHANCE.fullmatch(item.match["head"])
+            or CONDITION.search(item.match["head"].replace(":", " "))
+            or unquoted(value := item.value(text)) != value
             or AFTER.search(text, item.start, item.end)
             or BEFORE.match(text[item.start : item.end])
         )
@@ -103,7 +109,7 @@ def _is_foreign(item: Part, text: str) -> bool:
         said = text[item.start : item.end]
         named = item.match["name"].lower() not in (item.kind, "ω", "δ") or item.match["sep"] != ":"
         return named or (said.endswith(".") and item.kind != "steps") or bool(item.kind == "angle" and _RADIANS.search(said))
-    return item.kind not in ("blank", "ignore", "more")
+    return item.kind not in ("blank", "ignore", "more", "value")
 
 
 def systems_in_lines(text: str, source: str = "") -> list[Found]:
@@ -144,6 +150,7 @@ def systems_in_lines(text: str, source: str = "") -> list[Found]:
         _take_said(system, prose)
         _take_prose(system, prose)
         _take_turns(system, text)
+        _take_scales(system, text)
         _take_chance(system, text)
     return [system for system in systems if system.axiom or system.rules]
 
@@ -269,8 +276,9 @@ _SAID_AXIOM = re.compile(
     re.IGNORECASE,
 )
 _SAID_RULE = re.compile(
-    rf"replac(?:e|ing)[ ](?:every|each|all|any)[ ]?[\"'`]?([A-Za-z0-9])[\"'`]?s?"
+    rf"replac(?:e|ing)[ ](?:(?:every|each|all|any)[ ])?[\"'`]?([A-Za-z0-9])[\"'`]?s?"
     rf"[ ](?:with|by)[ ](?:the[ ](?:word|string)[ ])?{_W}"
+    rf"|(?:,|\band)[ ](?:(?:every|each)[ ])?[\"'`]?([A-Za-z0-9])[\"'`]?[ ](?:with|by)[ ]{_W}"
     rf"|(?:every|each|jedes|chaque|cada|ogni)[ ][\"'`]?([A-Za-z0-9])[\"'`]?"
     rf"[ ](?:becomes|is[ ]replaced[ ](?:by|with)|wird[ ]durch|par|por|con)[ ]{_W}",
     re.IGNORECASE,
@@ -281,8 +289,10 @@ def _take_said(found: Found, prose: Sequence[Passage]) -> None:
     """An axiom and rules that stand in sentences, where no list has any."""
     for each in prose if not found.rules else ():
         for match in _SAID_RULE.finditer(each.text):
-            first = 1 if match[1] else 3
-            if any(rule.head.at == each.part(*match.span(first)).at for rule in found.rules):
+            first = next(index for index in (1, 3, 5) if match[index])
+            if (first == 3 and not found.rules) or any(
+                rule.head.at == each.part(*match.span(first)).at for rule in found.rules
+            ):
                 continue
             found.rules.append(Rule(each.part(*match.span(first)), (each.part(*match.span(first + 1)),)))
     heads = {rule.head.text for rule in found.rules}
@@ -401,6 +411,21 @@ def _take_turns(found: Found, text: str) -> None:
         found.notes.append(f'As the text says, brackets turn, too: "[" is read as [{there} and "]" as ]{back}.')
 
 
+_SAID_SCALE = re.compile(
+    rf"(?:^|(?<=[\s\"'`(]))(?P<sign>[<>])[\"'`)]?[ ]?{_MEANS}"
+    r"(?:the[ ])?(?:line[ ]|step[ ])?(?:scal|multipl|shorten|shrink|length|size)[a-z]*+[^\n\d<>]{0,40}?(?P<factor>\d?\.\d+|\d)",
+    re.IGNORECASE | re.MULTILINE,
+)
+
+
+def _take_scales(found: Found, text: str) -> None:
+    """What sentences say of < and > as factors of lengths."""
+    for match in _SAID_SCALE.finditer(text):
+        made = f"@Di({float(match['factor']):g})"
+        found.signs = {**found.signs, match["sign"]: made}
+        found.notes.append(f"As the text says, {match['sign']} is read as {made}: lengths are multiplied by the number.")
+
+
 def _indent(text: str, item: Part) -> int:
     """How many blanks stand before the line of a part."""
     line = text[text.rfind("\n", 0, item.start) + 1 :]
@@ -509,9 +534,16 @@ _WRITTEN = re.compile(
 """What one takes for a rule."""
 
 
+_CONDITION_BEFORE = re.compile(r"[ \t]*+(?:(?:if|when|for)[ ])?([A-Za-z]\w*+[ ]?(?:[<>]=?|==)[ ]?[\w.]++)[ ]?:[ \t]*\Z")
+
+
 def _check_left_out(text: str, items: Sequence[Part]) -> None:
     """Refuse a line among the parts that looks like a rule and is none."""
     parts = [index for index, item in enumerate(items) if item.kind == "rule"]
+    for match in (items[index].match for index in parts):
+        if match and (condition := _CONDITION_BEFORE.match(text, text.rfind("\n", 0, match.start()) + 1, match.start())):
+            hint = 'A condition is written between ":" and the arrow, as in "A(t) : t < 5 -> B".'
+            raise ModelSyntaxError('A ":" is missing before the condition', text, *condition.span(1), hint)
     for item in items[parts[0] : parts[-1] + 2] if parts else items:
         line = text[item.start : item.end].strip()
         if item.kind == "" and _WRITTEN.fullmatch(line) and not re.search(r"[a-z]{3}", line):
@@ -550,7 +582,7 @@ def is_other(text: str) -> bool:
     """
     if ANY_ARROW.search(text) or OWN_FRAME.search(text) or _OWN_STATEMENT.search(text):
         return False
-    lines = [line for line in text.splitlines() if line.strip() and not is_word(line)]
+    lines = [line for line in text.splitlines() if line.strip() and ("," in line or not is_word(line))]
     return bool(lines) and (any(map(_SENTENCE.search, lines)) or not any(map(_NAMED.match, lines)))
 
 
@@ -637,6 +669,10 @@ def _system(text: str, items: Sequence[Part]) -> Found:
         if item.match and item.kind not in ("rule", "") and (program := program_of(item.match["name"])):
             found.signs = {**program["signs"], **found.signs}
             absent = program.get("absent", {})
+    used = "".join(re.findall(r"\([^()]*\)", "".join(part.text for rule in found.rules for part in (rule.head, *rule.tail))))
+    for match, at in ((item.match, item.start) for item in items if item.kind == "value" and item.match):
+        if re.search(rf"\b{match['name']}\b", used):
+            found.lines.append(Passage(f"{match['name']} = {match['number']}", at, False))
     found.rules = _with_chances(found.rules)
     _give_rest(found)
     found.notes += _told_sums(found.rules)

@@ -342,7 +342,13 @@ def systems_of(whole: Group, text: str) -> list[Found]:
     _finish(found, text)
     _take_choices(found, text)
     if found.rules and not found.axiom:
-        _take_unnamed_axiom(whole, found)
+        if len(ordered := [*_in_order(whole, text)]) > 1:
+            return ordered
+        for one in ordered:
+            found.axiom, found.angle, found.steps = one.axiom, found.angle or one.angle, found.steps or one.steps
+            found.notes += one.notes
+        if not ordered:
+            _take_unnamed_axiom(whole, found)
     if found.rules and not found.angle and (angle := _DEGREES.search(text)):
         found.angle = Fraction(angle[1] or angle[2] or angle[3]), Passage(angle[0], angle.start(), False)
     if found.axiom and not found.rules and text[found.axiom[0].at - 1] not in "\"'`":
@@ -369,6 +375,48 @@ def _finish(found: Found, text: str) -> None:
         if _NAMED_AFTER.fullmatch(text, head.at - 1, head.at + 1) and head.text not in word and capital in word:
             found.rules[index] = replace(rule, head=Passage(capital, head.at, False))
             found.notes.append(f"The rule that is named after {head.text} is that of {capital}.")
+
+
+_SHORT_NUMBER = re.compile(r"(\d{1,6}(?:\.\d{1,9})?)f?")
+_MOST_MEMBERS = 8
+
+
+def _in_order(group: Group, text: str) -> Iterator[Found]:
+    """The systems that are lists of an axiom, rules and numbers: ("F", {"F": "F+F"}, 60, 4)."""
+    groups = [(_name(entry), term) for entry in group.entries for term in entry.terms if isinstance(term, Group)]
+    for name, term in groups:
+        members = [entry.terms[0] for entry in term.entries if len(entry.terms) == 1 and not entry.key]
+        found = Found(name=name)
+        if len(members) == len(term.entries) <= _MOST_MEMBERS:
+            _take_in_order(members, found, text)
+        if found.axiom:
+            _finish(found, text)
+            yield found
+        else:
+            yield from _in_order(term, text)
+
+
+def _take_in_order(members: list[Term | Group], found: Found, text: str) -> None:
+    """Take in the members of a list, if one is an axiom; of two numbers the greater is the angle."""
+    words = [each for each in members if isinstance(each, Term) and each.kind == "text"]
+    if not words:
+        return
+    for each in members:
+        if isinstance(each, Group):
+            _gather(each, found, text, True)
+    heads = {rule.head.text for rule in found.rules}
+    axioms = [each for each in words if is_word(each.text) and not heads.isdisjoint(each.text)]
+    terms = [(each, match) for each in members if isinstance(each, Term) and (match := _SHORT_NUMBER.fullmatch(each.text))]
+    numbers = sorted(((Fraction(match[1]), each.passage) for each, match in terms), key=lambda number: -number[0])
+    if len(axioms) != 1 or len(numbers) > 2:
+        return
+    found.axiom = (axioms[0].passage,)
+    found.name = next((each.text for each in words if each not in axioms), found.name)
+    found.angle = numbers[0] if numbers else None
+    found.steps = (int(numbers[1][0]), numbers[1][1]) if len(numbers) == 2 else None
+    found.notes.append(f'"{axioms[0].text}" is read as the axiom.')
+    for name, (_, passage) in zip(("angle", "number of steps"), numbers, strict=False):
+        found.notes.append(f"{passage.text} is read as the {name}.")
 
 
 _NAMED_AFTER = re.compile(r"[_.-][a-z]")

@@ -30,7 +30,10 @@ _LABEL = (
 )
 _OWN = r"(?:[A-Za-z]\w{0,15}|\d|[-+](?!→))"
 _SIDE = r"[^\s<>:=,;()]{1,20}(?:\([^()\n]{0,60}\))?"
-_CONDITION = r":(?![:=])(?:[^\n=→<>!]|[<>=!]=|[<>!=](?=[^=\n]*[^-=]=(?!=)|[^=\n]*(?:->|→))){1,100}?"
+_CONDITION = (
+    r"(?:\{[^{}\n→]{1,100}\}|(?::(?![:=])|(?:if|when)[ \t])"
+    r"(?:[^\n=→<>!{]|[<>=!]=|[<>!=](?=[^=\n]*[^-=]=(?!=)|[^=\n]*(?:->|→))){1,100}?)"
+)
 _HEAD = (
     rf"(?:{_SIDE}{BLANKS}<{BLANKS})?[\"']?{_OWN}[\"']?{BLANKS}(?:\([^()\n]{{0,80}}\))?"
     rf"(?:{BLANKS}>{BLANKS}{_SIDE})?(?:{BLANKS}{_CONDITION})?"
@@ -39,7 +42,7 @@ _HEAD_ALONE = re.compile(_HEAD)
 _CHANCE = r"(?:\d{1,3}(?:\.\d+)?\s?%|0?\.\d+|\(\d{1,3}\.?\d*\s?%\)|\(?\d{1,3}/\d{1,3}\)?)"
 _RULE = (
     rf"(?:(?P<label>{_LABEL}){BLANKS})?(?:(?P<first>{_CHANCE}|\(0?\.\d+\)){BLANKS}:?{BLANKS})?(?P<head>{_HEAD}){BLANKS}"
-    rf"(?:(?<=[ \t])(?P<over>{_CHANCE}){BLANKS}|-{{1,2}}{BLANKS}(?P<within>{_CHANCE}|\(0?\.\d+\)){BLANKS}(?=-*>|→))?"
+    rf"(?:(?<=[ \t])(?P<over>{_CHANCE}){BLANKS}|[-=]{{1,2}}{BLANKS}(?P<within>{_CHANCE}|\(0?\.\d+\)){BLANKS}(?=[-=]*>|→))?"
     rf"(?P<arrow>-*{ARROW}|WORDS|=(?!=)(?![ \t]*\d+(?:\.\d+)?[ \t]*(?:$|[,;:)]))(?![^\n,;]*(?:->|→)))"
 )
 AFTER = re.compile(
@@ -79,8 +82,8 @@ _LEADING = re.compile(rf"(?:{_LEAD}){{1,3}}")
 _TRIPLE = re.compile(r"[A-Z][ \t]*=[ \t]*[(⟨<][ \t]*\{[^{}\n]*\}[ \t]*,(?P<axiom>[^,{}\n]+),[ \t]*(?:(?=\{)|[A-Z][ \t]*[)⟩>])")
 """An L-system as a triple of its alphabet, its axiom and its rules."""
 _BULLET = re.compile(
-    r"[ \t]*(?:[*•▪‣·°][ \t]+(?!<)"  # an open bullet is taken for a sign of degrees
-    r"|-[ \t]+(?=[A-Za-zΑ-ωА-я\"'][^<\n]*(?:[:=→]|->))|\d{1,2}(?:\.\d{1,2})*[.)][ \t]+|[a-z]\)[ \t]+)*"
+    r"[ \t]*(?:[*•▪‣·°☀-➓🌀-🫿][ \t]+(?!<)"  # an open bullet is taken for a sign of degrees
+    r"|-[ \t]+(?=[A-Za-zΑ-ωА-я\"'][^<\n]*(?:[:=→]|->))|\d{1,2}(?:\.\d{1,2})*[.)][ \t]+|(?:[a-z]|\([ivx]{1,4})\)[ \t]+)*"
 )
 _SIGNS_ONLY = re.compile(r"[A-Za-z0-9+\-&^\\/|\[\]{}$!'\"#~;.%@<>_?*, \t]+")
 _RUN = re.compile(r"[A-Za-z]{2,}")
@@ -124,7 +127,7 @@ def _rules() -> re.Pattern[str]:
 _COLON_RULE = re.compile(
     rf"(?:(?P<label>{_LABEL}|[Rr](?:ule|egel)(?=[ ][A-Za-z][ \t:])){BLANKS})?"
     rf"(?P<first>x)?(?P<over>x)?(?P<within>x)?(?P<head>[\"']?(?:[A-Za-z]|\d|[-+])[\"']?){BLANKS}"
-    rf"(?P<arrow>:|(?![-=]{{1,3}}>)(?=[^\s:]{{0,40}}?[-+\[])){BLANKS}"
+    rf"(?P<arrow>[:>]|(?![-=]{{1,3}}>)(?=[^\s:]{{0,40}}?[-+\[]|[A-Z]{{2,40}}+(?!\w))){BLANKS}"
 )
 """A rule with a colon for its arrow, behind a label or under a heading; or with none: rule F F+F."""
 
@@ -184,7 +187,7 @@ def parts_in_line(text: str, start: int, end: int, line: int, under_rules: bool)
                 continue
         if at < end and (at == start or not within[until - start]) and (not begun or at >= begun[-1][1].start):
             item = _item_at(text, at, end, line, bool(begun), under_rules)
-            if item and not (item.match and item.match.re is _BARE_ANGLE and begun[-1][1].kind != "rule"):
+            if item and not (item.match and item.match.re is _BARE_ANGLE and begun and begun[-1][1].kind != "rule"):
                 begun.append((until, item))
                 if item.kind == "rules" and (rule := _under(text, item)):
                     begun.append((item.start, rule))
@@ -196,6 +199,7 @@ def parts_in_line(text: str, start: int, end: int, line: int, under_rules: bool)
 def _is_named(text: str, at: int, end: int) -> bool:
     """Whether a part with a name begins at an offset, or a rule with an arrow."""
     named, rule = fields()[0].match(text, at, end), _rules().match(text, at, end)
+    rule = rule or (_rules().match(text, named.end(), end) if named else None)
     return (named is not None and len(named["name"]) > 4) or (rule is not None and rule["arrow"] not in ("=", ":="))
 
 
@@ -246,18 +250,29 @@ def _item_at(text: str, at: int, end: int, line: int, later: bool, under_rules: 
     pattern, kinds = fields()
     named = pattern.match(text, at, end)
     rule = _rule_at(text, at, end, line, under_rules)
-    if later and _BARE_ANGLE.match(text, at, end):
+    if (later or _LONE_ANGLE.fullmatch(text, at, end)) and _BARE_ANGLE.match(text, at, end):
         return Part("angle", at, end, _BARE_ANGLE.match(text, at, end), line)
     if named and not (rule and rule.match and rule.match["label"]):
         kind = kinds[re.sub(r"[ _-]|(?<!\d)\d++$", "", named["name"].lower())]
         kind = _ALIASES.get(named["alias"] or "", kind) if kind == "other" else kind
         if _possible(kind, named, text[named.end() : end], rule, later):
             return Part(kind, named.end(), end, named, line)
-    return rule
+    value = _VALUE.match(text, at, end)
+    return rule or (Part("value", value.start("number"), end, value, line) if value else None)
+
+
+_VALUE = re.compile(
+    r"(?:(?:where|wobei)[ ])?(?P<name>[A-Za-z]\w{0,15})[ \t]*+(?P<sep>=)[ \t]*+"
+    r"(?P<number>\d++(?:\.\d++)?)(?=[ \t]*+(?:[,;.]*+[ \t]*+$|[,;][ \t]))",
+    re.MULTILINE,
+)
+"""A name with its value, which may be a constant."""
 
 
 _BARE_ANGLE = re.compile(r"(?P<name>)(?P<sep>)(?<!\d[.,])(?=\d{1,3}(?:[.,]\d+)?[ ]?(?:°|degrees|deg\b))")
 """An angle without a name, behind a rule."""
+_LONE_ANGLE = re.compile(r"\d{1,3}(?:[.,]\d+)?[ ]?(?:°|degrees|deg\b)[.]?")
+"""The same, alone on a line."""
 
 
 def _rule_at(text: str, at: int, end: int, line: int, under_rules: bool) -> Part | None:
@@ -266,6 +281,7 @@ def _rule_at(text: str, at: int, end: int, line: int, under_rules: bool) -> Part
     if (
         rule
         and _can_be_replaced(rule)
+        and not DERIVATION.match(text, rule.start("arrow"), end)
         and not (
             rule["arrow"] in ("=", ":=")
             and (ANY_ARROW.search(text, rule.end(), end) or _CALCULATION.fullmatch(text[rule.end() : end].strip(" \t)")))
@@ -281,7 +297,11 @@ def _rule_at(text: str, at: int, end: int, line: int, under_rules: bool) -> Part
     ):
         return Part("rule", rule.end(), end, rule, line)
     colon = _COLON_RULE.match(text, at, end)
-    if colon is None or not (colon["arrow"] or (colon["label"] or "")[:4].lower() in ("rule", "rege")):
+    if (
+        colon is None
+        or not (colon["arrow"] or (colon["label"] or "")[:4].lower() in ("rule", "rege"))
+        or (colon["arrow"] == ">" and not (colon["label"] or under_rules))
+    ):
         return None
     further = _FURTHER.search(text, colon.end(), end)
     tail = text[colon.end() : further.start() if further else end].strip(" \"'")
@@ -292,6 +312,8 @@ def _rule_at(text: str, at: int, end: int, line: int, under_rules: bool) -> Part
     return None
 
 
+DERIVATION = re.compile(rf"(?:⇒|={{1,2}}>){BLANKS}[\w+\-\[\]]+{BLANKS}(?:⇒|={{1,2}}>)")
+"""Two arrows with a word between them: the words of a derivation, B ⇒ A ⇒ AB."""
 _FURTHER = re.compile(rf"[,;]{BLANKS}(?={_COLON_RULE.pattern})".replace("?P<", "?P<_"))
 """Where another rule with a colon begins."""
 ANY_ARROW = re.compile(ARROW)
@@ -357,7 +379,7 @@ def _possible(kind: str, named: re.Match[str], value: str, rule: Part | None, la
         return (
             (bool(sep) and not short and rule is None)
             or not value.strip()
-            or (sep != "" and bool(re.match(r"[ \t]*[{(]", value)))
+            or (sep != "" and bool(re.match(r"[ \t]*(?:[A-Z][ \t]*=[ \t]*)?[{(]", value)))
             or (not short and _rules().match(value.strip(" \t(\"'")) is not None)
         )
     if kind == "axiom":

@@ -138,8 +138,8 @@ def read_found(text: str, name: str | None = None) -> LSystem | None:
     for form in FORMATS.values():
         before, systems = _found(form, text)
         most = max((len(found.rules) for found in systems), default=0)
-        quoted = form is DATA and len(systems) == 1 and _BARE_RULE.search(before.text)
-        if quoted and len(others := _found(LIST, text)[1]) == 1 and len(others[0].rules) > most:
+        quoted = form is DATA and len(systems) == 1 and (systems[0].assumed or _BARE_RULE.search(before.text))
+        if quoted and len(others := _found(LIST, text)[1]) == 1 and len(others[0].rules) > most and others[0].axiom:
             continue  # some words alone are in quotation marks
         if any(found.complete and not (found.assumed and most < rules) for found in systems):
             try:

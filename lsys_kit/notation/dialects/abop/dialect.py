@@ -50,6 +50,9 @@ def _finish(draft: Draft) -> LSystem:
     """The system with names segmented into letters where they were written together, with a note on each."""
     _resolve_deferred(draft)
     check_colons(draft)
+    for rule in draft.sections.get("productions", ()):
+        if len(rule.predecessors) > 2 and rule.predecessors[0].symbol == "'" == rule.predecessors[-1].symbol:
+            raise problem("quoted symbol", rule.at)
     if table := _ROW.search(draft.source):
         raise problem("row of a table", table.span(1))
     tails = (line.replace("→", "->").partition("->")[2] for line in without_comments(draft.source).splitlines())

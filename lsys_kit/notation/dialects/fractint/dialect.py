@@ -124,7 +124,7 @@ def _number(token: Token, digits: str) -> Number:
 _SAID = re.compile(r"angle(?:\s*=)?\s*\d++(?!\.\d)|axiom(?:\s*=\s*|\s+)[^\s:=]", re.IGNORECASE)
 """A line that gives an angle or an axiom, without a colon."""
 _OTHER = re.compile(
-    r"(?![^\s=]\s*=(?!\s*\{)|axiom|angle|(?:theta|alpha)\s*+(?:=\s*+)?(?:pi\b|[0-6]?\.\d|[0-6]\b)).*?(?:->|→|⟶|::=|:\s|\\rightarrow|\w{3}\s*=)|axiom\s*=\s*AXIOM"
+    r"(?![^\s=]\s*=(?!\s*\{)|axiom|angle|(?:theta|alpha)\s*+(?:=\s*+)?(?:pi\b|[0-6]?\.\d|\d{1,3}\b)).*?(?:->|→|⟶|::=|:\s|\\rightarrow|\w{3}\s*=)|axiom\s*=\s*AXIOM"
     r"|\S[ ](?-i:[a-z]{4,})[ ]|\w++\s*+=\s*+\"",
     re.IGNORECASE,
 )
@@ -149,6 +149,7 @@ def _finish(draft: Draft) -> LSystem:
     _check(draft, {*said})
     draft.settings |= {"angle": said["angle"][0], "heading": said["heading"][0] if "heading" in said else Number(0)}
     _note_angle(draft, said["angle"])
+    _note_digits(draft)
     draft.sections["productions"] = _joined(draft)
     return build_system(draft)
 
@@ -168,6 +169,18 @@ def _note_angle(draft: Draft, said: tuple[Number, tuple[int, int]]) -> None:
         draft.notes.append(
             f'"Angle {parts}" is a turn of {float(angle.value):.4g} degrees: 360 divided by {parts}. '
             f'For {parts} degrees write "angle: {parts}" and "axiom: ...", and each rule with "->".'
+        )
+
+
+def _note_digits(draft: Draft) -> None:
+    """Say which digits are passed over: elsewhere they count, or number colours."""
+    rules = [record for kind, record, _ in draft.deferred if kind == "rule"]
+    words = chain(draft.axiom or (), *(rule.successor for rule in rules))
+    heads = {rule.predecessor.symbol for rule in rules}
+    if digits := sorted({each.symbol for each in flat(words) if each.symbol.isdigit()} - heads):
+        draft.notes.append(
+            f"Fractint passes over digits but behind @, C, <, >, \\ and /: {', '.join(digits)}. "
+            'What is repeated is written out, as in "++".'
         )
 
 

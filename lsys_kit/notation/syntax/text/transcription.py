@@ -103,9 +103,11 @@ _SETTING_NAME = r"(?i:axiom|angle|heading|steps|alphabet)"
 _SETTINGS = re.compile(rf"(?:^|[,;])[ \t]*+{_SETTING_NAME}[ \t]*+(=)(?!=)")
 """Settings with the sign of a constant, as many pages on the web have them."""
 _DEGREES = re.compile(r"[ \t]*+(?i:angle|heading)[ \t]*+[:=][ \t]*+[\d./]++([ \t]*+(?:°|degrees?\b|deg\b))[ \t]*+$")
+_ANGLE_ALONE = re.compile(r"[ \t]*+(\d{1,3}(?:\.\d++)?)[ ]?(?:°|degrees|deg)[.]?[ \t]*+")
+_ANGLE_SAID = re.compile(r"angle|δ|delta", re.IGNORECASE)
 _STEPS = re.compile(r"\bn[ \t]*+=")
 _DELTA_IN_LETTERS, _DELTA_WORD = re.compile(r"(?<!\\)\bdelta[ \t]*+="), re.compile(r"\bdelta\b")
-_N = re.compile(r"\bn\b")
+_N, _PARAMETER_N = re.compile(r"\bn\b"), re.compile(r"[(,][ \t]*+n[ \t]*+[,)]")
 _NAMED = re.compile(r"[ \t]*+\\?[A-Za-z_ωδ][\w ]*+(?>(?:\([^()]*+\))?)[ \t]*+[:=]|[ \t]*+#")
 _DEFINED = re.compile(r"([ \t]*+#[ \t]*+define[ \t]++)(\w+)([ \t]++)\S")
 _NEIGHBOURS = re.compile(r"[ \t]*+(#[ \t]*+)(?:ignore|consider)\b", re.IGNORECASE)
@@ -158,7 +160,7 @@ _SIGNS_OF_PRINT = (
     re.compile(r"=[ \t]*+[\d.]++[ \t]*+[,;]"),
     re.compile(rf"[./]\d++[ \t]*+\)?+[ \t]*+(?:{_ARROW})"),
     re.compile(r"\.\d++\)[ \t]*+(?:\n|\Z)"),
-    re.compile(r"\.[ \t]*+(?:\n|\Z)"),
+    re.compile(r"[.;,][ \t]*+(?:\n|\Z)"),
     re.compile(r"→(?<=[-−–—]→)"),
     re.compile(r"\n[ \t]*+→"),
     re.compile(rf"\n[ \t]*+{_SETTING_NAME}[ \t]*+(?:=(?!=)|:[^\n]*deg)"),
@@ -189,7 +191,7 @@ def _transcript(source: str) -> Transcript:
     lines = edited(source, [*headings(plain, notes), *typesetting(plain), *subscripts(plain, "_")], notes)
     typed = long_arrows(_with_typed_signs(lines.text))
     listing = _Listing(without_comments(typed))
-    edits = [*listing.settings(), *listing.rules(), *listing.letters(), *listing.digits()]
+    edits = [*listing.ends(), *listing.settings(), *listing.rules(), *listing.letters(), *listing.digits()]
     return edited(lines, edits, listing.notes, typed)
 
 
@@ -240,6 +242,12 @@ class _Line(NamedTuple):
         return self.start + len(self.text.rstrip())
 
 
+def _names_n(line: _Line) -> bool:
+    """Whether a line with an n sets it, or has it as a parameter of its own."""
+    set_here = _STEPS.search(line.text) is not None and line.arrow is None
+    return set_here or (line.arrow is not None and _PARAMETER_N.search(line.text, 0, line.arrow.start()) is not None)
+
+
 class _Listing:
     """The lines of a text without its comments, and the edits that its printed form asks for."""
 
@@ -254,6 +262,7 @@ class _Listing:
         self.labelled = any(_LABEL.match(line.text) or _OMEGA.match(line.text) for line in self.lines)
         self.printed = self.labelled or bool(_DELTA.search(plain))
         self.first = next((index for index, line in enumerate(self.lines) if line.arrow), len(self.lines))
+        self.counted = self.printed and all(map(_names_n, (line for line in self.lines if _N.search(line.text))))
         self.asides = {*self._asides()} if self.printed else set()
         self.notes: list[str] = []
 
@@ -276,6 +285,14 @@ class _Listing:
                     rule = pending(rule + line.text)
                 else:
                     yield index
+
+    def ends(self) -> Iterator[Edit]:
+        """The same sign at the ends of all lines, perhaps but the last: it separates statements, and is no command."""
+        for sign in ",;":
+            ending = [line.end for line in self.lines if line.text.rstrip().endswith(sign)]
+            if len(ending) > 1 and all(line.end in ending for line in self.lines[:-1]):
+                self.notes.append(f'The "{sign}" at the ends of lines is left out.')
+                yield from (Edit(end - 1, end, "") for end in ending)
 
     def settings(self) -> Iterator[Edit]:
         """Numbers on one line, constants and inclusions as cpfg has them, and an axiom that is not called so."""
@@ -319,7 +336,7 @@ class _Listing:
             self.notes.append('"delta" is read as the angle.')
             yield Edit(line.start + angle.start(), line.start + angle.end(), "angle:")
         steps = _STEPS.search(line.text)
-        if steps and self.printed and sum(1 for _ in islice(_N.finditer(self.plain), 2)) == 1:
+        if steps and self.counted:
             self.notes.append('"n" is read as the number of steps.')
             yield Edit(line.start + steps.start(), line.start + steps.end(), "steps:")
 
@@ -362,6 +379,11 @@ class _Listing:
         yield from self._chances_behind()
         for index, line in enumerate(self.lines):
             arrow = line.arrow
+            if index in self.asides and (angle := _ANGLE_ALONE.fullmatch(line.text)) and not _ANGLE_SAID.search(self.plain):
+                self.notes.append(f'"{line.text.strip()}" is read as the angle.')
+                yield Edit(line.start, line.start + angle.start(1), "angle: ")
+                yield Edit(line.start + angle.end(1), line.start + len(line.text), "")
+                continue
             if index in self.asides:
                 self.notes.append(left_out(line.text))
                 yield Edit(line.start, line.end, "")

@@ -34,6 +34,8 @@ _NO_MORE = re.compile(
 _MARGIN = re.compile(r"^(?>(?:[ \t>]|(?://|[#;%])(?=[ \t]))*)(?=\S)", re.MULTILINE)
 """What stands before a line: blanks, a sign for each time that it was quoted in an answer to a letter, that of a comment."""
 _END_OF_LINE = re.compile(r"(?<![ \t])[ \t]++$", re.MULTILINE)
+_CONTINUED = re.compile(r"(?<!\\)\\[ ]?\n[ \t]*+(?=[^\n:=<>→\\]++(?:\\[ ]?)?(?:\n|\Z))")
+"""Where a line goes on below, as in programs."""
 _DECIMALS = {"¼": ".25", "½": ".5", "¾": ".75"}
 """Such fractions behind a digit."""
 _LONG_DASH = re.compile(r"(?<=[\w)*])[ \t]*+[-−–—]{1,2}(?=→)")
@@ -70,8 +72,10 @@ def keyboard_signs(source: str) -> Transcript:
     'F-F → "G"\\n'
     """
     text = long_arrows(source.translate(_SIGNS).translate(_SUBSCRIPTS).replace("\r", " "))
-    edits = [*map(_plain, _NO_MORE.finditer(source)), *without_margin(text)]
-    edits += [Edit(*match.span(), "") for match in _END_OF_LINE.finditer(text)]
+    minus = {match.start() for match in _HYPHEN.finditer(source)} if not _MINUS.search(text) else set()
+    edits = [Edit(*each.span(), "-") if each.start() in minus else _plain(each) for each in _NO_MORE.finditer(source)]
+    edits += without_margin(text)
+    edits += [Edit(*match.span(), "") for pattern in (_END_OF_LINE, _CONTINUED) for match in pattern.finditer(text)]
     if not source.isascii():
         edits += [Edit(*match.span(), f"_{unicodedata.normalize('NFKC', match[0])}") for match in _LETTERS_BELOW.finditer(text)]
     if "&" in source:
@@ -122,6 +126,10 @@ def _tag(text: str, tag: re.Match[str]) -> str:
     if tag[2].lower() not in _ENDS:
         return ""
     return " ; " if text.rfind("|", max(0, tag.start() - 200), tag.start()) > text.rfind("\n", 0, tag.start()) else "\n"
+
+
+_MINUS, _HYPHEN = re.compile(r"-(?![->])"), re.compile("(?<![a-zß-ÿ])\u00ad(?!\\s|\\Z)")
+"""A minus sign, and what has no other meaning where a text has none: fonts have the sign that parts a word for it."""
 
 
 def _plain(match: re.Match[str]) -> Edit:
