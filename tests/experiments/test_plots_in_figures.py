@@ -91,6 +91,7 @@ def test_names_of_curves_stand_above_the_axis_apart_and_in_the_order_of_their_cu
         ("axiom: A B C\nA -> A A\nB -> B B", "A = B, C = 1"),
         ("axiom: A\nA -> A B\nB -> B B", "A = 1, B"),
         ("axiom: A B B\nA -> A A\nB -> B B", "A, B"),
+        ("axiom: S\nS -> A B B\nB -> B B", "S, A, B"),
     ],
 )
 def test_curves_that_are_equal_are_drawn_once_and_named_together(rules, names):

@@ -352,17 +352,16 @@ class CurveChart(Chart):
 
 
 def _common_label(curves: Sequence[Curve]) -> str:
-    """The names of curves in one line: symbols as F = L, or F ≈ L if they differ a little, with the value that they keep from
-    the first step on; others with commas."""
+    """The names of curves in one line: symbols as F = L, or F ≈ L if they differ a little, with the value that they always
+    have; others with commas."""
     first, labels = curves[0], [curve.label for curve in curves]
-    values = {y for _, y in first.points[1:]}
+    values = {y for _, y in first.points}
     if any("=" in label or "$" not in label for label in labels):
         return ", ".join(labels)
     same = all(curve.points == first.points for curve in curves)
     signs = ["=" if curve.points == first.points else "≈" for curve in curves[1:]]
     joined = " ".join((labels[0], *(f"{sign} {label}" for sign, label in sorted(zip(signs, labels[1:], strict=True)))))
-    keeps = first.label and same and len(first.points) > 2 and len(values) == 1
-    return f"{joined} = {tick_text(*values)}" if keeps else joined
+    return f"{joined} = {tick_text(*values)}" if same and len(values) == 1 else joined
 
 
 ROW, BAR, LEAST_BAR = 44, 0.72, 4
