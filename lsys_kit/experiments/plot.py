@@ -242,7 +242,8 @@ def _is_steep(curves: Sequence[Curve]) -> bool:
     for curve in curves:
         sums.update(dict(curve.points))
     seen = [*dropwhile(lambda value: value <= 0, (sums[step] for step in sorted(sums)))]
-    return len(seen) > 2 and all(after >= STEEP * before for before, after in pairwise(seen))
+    hidden = any(value < 0 for curve in curves for _, value in curve.points)
+    return len(seen) > 2 and not hidden and all(after >= STEEP * before for before, after in pairwise(seen))
 
 
 def _needs_rows(curves: Sequence[Curve]) -> bool:

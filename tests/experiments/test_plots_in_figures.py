@@ -129,6 +129,12 @@ def test_what_grows_fourfold_at_each_of_some_steps_is_on_a_logarithmic_scale_unl
     assert "logarithmic" in repr(plot(model, n, log=True))
 
 
+def test_what_is_negative_stands_on_no_logarithmic_scale_by_itself():
+    model = read("axiom: A\nA -> A A A A A")
+    assert "logarithmic" in repr(plot(model, 3, lambda run: 5 ** len(run)))
+    assert "logarithmic" not in repr(plot(model, 3, lambda run: 5 ** len(run) if len(run) > 1 else -1))
+
+
 def test_where_a_count_is_0_a_logarithmic_line_is_broken():
     ax = figure(plot(system("ABOP-1.19"), 2))
     assert [[isnan(y) for y in line.get_ydata()] for line in ax.lines] == [[False, True, False], *4 * [[True, False, False]]]
@@ -149,7 +155,9 @@ def test_what_curves_hardly_show_stands_in_rows_with_its_numbers(name):
     assert isinstance(shown.chart, RowsChart)
     for text in texts:
         assert shown.svg.count(f">{text}<") >= texts.count(text)
-    assert len(figure(shown).patches) == sum(len(curve.points) for curve in shown.chart.curves)
+    ax = figure(shown)
+    assert len(ax.patches) == sum(len(curve.points) for curve in shown.chart.curves)
+    assert all(label.get_text().endswith(tuple(texts)) and " " in label.get_text() for label in ax.get_yticklabels())
     assert "row" in repr(shown)
 
 

@@ -397,9 +397,9 @@ class RowsChart(Chart):
         return left, 24 + max(width(_summary(curve), SIZE - 1) for curve in self.curves), ABOVE, BELOW
 
     def paint(self, ax: Axes, size: float | None = SIZE) -> None:
-        """Draw the rows, the first on top."""
+        """Draw the rows, the first on top; in somebody's figure the values of each stand beside its name."""
         several = len({max(y for _, y in curve.points) for curve in self.curves}) > 1
-        words = f"{self.up.label}, each row on a scale of its own" if several else self.up.label
+        words = f"{self.up.label}, each row on a scale of its own" if several and size is not None else self.up.label
         set_paper(ax, self.across, self.up._replace(label=words), size)
         first, last = (choose(x for curve in self.curves for x, _ in curve.points) for choose in (min, max))
         left, right, _, _ = self.margins
@@ -408,7 +408,8 @@ class RowsChart(Chart):
             self._paint_row(ax, size, curve, -row, room)
         ax.set_xlim(first - 0.5, last + 0.5)
         ax.set_ylim(1 - len(self.curves), 1)
-        ax.set_yticks([-row for row in range(len(self.curves))], [curve.label for curve in self.curves], va="bottom")
+        names = [curve.label if size is not None else f"{curve.label} {_summary(curve)}".strip() for curve in self.curves]
+        ax.set_yticks([-row for row in range(len(names))], names, va="bottom")
 
     def _paint_row(self, ax: Axes, size: float | None, curve: Curve, foot: float, room: float) -> None:
         xs, ys = zip(*curve.points, strict=True)
