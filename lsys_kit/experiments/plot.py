@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from fractions import Fraction
-from itertools import islice
+from itertools import dropwhile, islice, pairwise
+from types import NoneType
 from typing import Any, NamedTuple
 
 from lsys_kit.budget import Task, counted
@@ -28,7 +30,7 @@ from lsys_kit.notation.model.cells import MapSystem
 from lsys_kit.notation.model.expressions import Name
 from lsys_kit.notation.model.modules import Module
 from lsys_kit.notation.model.system import LSystem, symbols
-from lsys_kit.pictures.plots.chart import Axis, Curve, CurveChart, Plot, Share, ShareChart, finite, name_label
+from lsys_kit.pictures.plots.chart import Axis, Chart, Curve, CurveChart, Plot, RowsChart, Share, ShareChart, finite, name_label
 from lsys_kit.pictures.plots.lettering import literal, mathematics
 from lsys_kit.pictures.style.labels import label_parts, place_parts, polar_symbols, steering_of, values_text
 from lsys_kit.pictures.style.palette import BLUE, SERIES, colour_of
@@ -37,6 +39,8 @@ from lsys_kit.worlds.derive import derive
 
 MOST_CURVES, DEFAULT_STEPS, MOST_STEPS = 6, 10, 5_000
 """The most kinds of modules that have curves of their own; the steps of a system that does not say how many; the most steps."""
+STEEP, MANY_TURNS, MANY_TURNING = 4, 3, 3
+"""The factor of every step from which on a scale is logarithmic; so many curves that turn so often are hard to follow."""
 MOMENTS = 360
 """At so many moments a timed system is measured, and just before and after so many divisions."""
 
@@ -46,7 +50,7 @@ def plot(
     n: object = None,
     measure: Asked | None = None,
     *,
-    log: bool = False,
+    log: bool | None = None,
     background: object = None,
     **choices: object,
 ) -> Plot:
@@ -66,7 +70,9 @@ def plot(
         has in the productions. By default how often each kind of module occurs, of several systems the length of their words,
         and of a timed system the width of the drawing, which is the length of a filament.
     log
-        Whether the scale is logarithmic, on which equal factors are equal distances.
+        Whether the scale is logarithmic, on which equal factors are equal distances. By default it is where all that is
+        counted grows at least fourfold at every step; and what curves hardly show (one step, numbers that stay, many that go up
+        and down) stands in rows of bars.
     background
         "light" or "dark" paper, "none", or a colour.
     **choices
@@ -96,14 +102,14 @@ def plot(
     >>> plot(derive(spread, 1)[-1], measure="c")
     1 curve of c, place in the word from 1 to 4, largest 4
     """
-    require(log, bool, 'True or False for "log"')
+    require(log, (bool, NoneType), 'True or False for "log"')
     if background is not None:
         return replace(plot(what, n, measure, log=log, **choices), theme=theme_from(background))
     with Task("The plot was not made"):
         if isinstance(what, Table):
             _refuse(choices, n, "A table has its steps and constants")
             column: Any = measure
-            return what.plot(column, log)
+            return what.plot(column, bool(log))
         if isinstance(what, Stages | Growth):
             _refuse(choices, None if isinstance(what, Stages) else n, "Its constants are those of the system it was made of")
             if measure is not None or log:
@@ -120,7 +126,7 @@ def _refuse(choices: Mapping[str, object], n: object, why: str) -> None:
         raise ModelNameError(f'{why}: there is no choice "{name}" here')
 
 
-def _curve_chart(what: object, n: object, measure: Asked | None, log: bool, choices: Choices) -> CurveChart:
+def _curve_chart(what: object, n: object, measure: Asked | None, log: bool | None, choices: Choices) -> Chart:
     if isinstance(what, Word):
         what = {"": what}
     if not isinstance(what, Mapping):
@@ -170,7 +176,7 @@ def _run(what: object, n: object, choices: Choices) -> Derivation | _Course:
     return derive(what, steps, **choices)
 
 
-def _along_words(words: Sequence[tuple[str, Any]], name: Asked | None, log: bool) -> CurveChart:
+def _along_words(words: Sequence[tuple[str, Any]], name: Asked | None, log: bool | None) -> CurveChart:
     """The curves of a parameter along some words."""
     if not isinstance(name, str):
         raise ModelValueError("Along a word one parameter is shown", hint='Name it as the productions do: measure="c".')
@@ -178,7 +184,7 @@ def _along_words(words: Sequence[tuple[str, Any]], name: Asked | None, log: bool
         Curve(_along(word, name), BLUE if len(words) == 1 else SERIES[place], label)
         for place, (label, word) in enumerate(words)
     )
-    return CurveChart(curves, Axis("place in the word", True), Axis(name_label(name), False, log))
+    return CurveChart(curves, Axis("place in the word", True), Axis(name_label(name), False, bool(log)))
 
 
 def _along(word: Word, name: str) -> tuple[tuple[float, float], ...]:
@@ -201,7 +207,7 @@ def _along(word: Word, name: str) -> tuple[tuple[float, float], ...]:
     return tuple((float(place), value) for (place, _), value in zip(found, values, strict=True))
 
 
-def _chart_of_runs(runs: Sequence[tuple[str, Derivation | _Course]], measure: Asked | None, log: bool) -> CurveChart:
+def _chart_of_runs(runs: Sequence[tuple[str, Derivation | _Course]], measure: Asked | None, log: bool | None) -> Chart:
     """The curves of some runs, of which one may be measured in several ways."""
     first, several = runs[0][1], len(runs) > 1
     course = isinstance(first, _Course)
@@ -224,7 +230,39 @@ def _chart_of_runs(runs: Sequence[tuple[str, Derivation | _Course]], measure: As
     if names == ["width"] and all(drawing_mode(run.states.system) is DrawingMode.FILAMENT for _, run in runs):
         up = "length of the filament"
     across = Axis("time $t$") if course else Axis(column_label("step"), True)
-    return CurveChart(tuple(curves), across, Axis(up, counts, log), unbroken=course)
+    if log is None and counts and not course and _needs_rows(curves):
+        return RowsChart(tuple(curves), across, Axis(up))
+    steep = not course and _is_steep(curves) if log is None else log
+    return CurveChart(tuple(curves), across, Axis(up, counts, steep), unbroken=course)
+
+
+def _is_steep(curves: Sequence[Curve]) -> bool:
+    """Whether all together grow so fast that on a linear scale all but the last two steps lie on the axis."""
+    sums = Counter[float]()
+    for curve in curves:
+        sums.update(dict(curve.points))
+    seen = [*dropwhile(lambda value: value <= 0, (sums[step] for step in sorted(sums)))]
+    hidden = any(value < 0 for curve in curves for _, value in curve.points)
+    return len(seen) > 2 and not hidden and all(after >= STEEP * before for before, after in pairwise(seen))
+
+
+def _needs_rows(curves: Sequence[Curve]) -> bool:
+    """Whether curves of counts show little: one step, no change after it, or several that go up and down."""
+    values = [[value for _, value in curve.points] for curve in curves]
+    if min(min(each) for each in values) < 0:
+        return False
+    turning = [each for each in values if _turns(each) >= MANY_TURNS]
+    return all(len({*each[1:]}) <= 1 for each in values) or len(turning) >= MANY_TURNING
+
+
+def _turns(values: Sequence[float]) -> int:
+    """How often numbers begin to rise or to fall.
+
+    >>> _turns([0, 1, 1, 0, 0, 1])
+    2
+    """
+    rises = [after > before for before, after in pairwise(values) if after != before]
+    return sum(before != after for before, after in pairwise(rises))
 
 
 def _name_label(name: str) -> str:
@@ -275,7 +313,9 @@ def _colour(name: str, system: LSystem, place: int, several: bool) -> str:
     return BLUE if not several and place == 0 else SERIES[place % len(SERIES)]
 
 
-def _map_chart(what: MapSystem | Development, n: Any, measure: object, log: bool, choices: Mapping[str, object]) -> CurveChart:
+def _map_chart(
+    what: MapSystem | Development, n: Any, measure: object, log: bool | None, choices: Mapping[str, object]
+) -> CurveChart:
     _refuse(choices, n if isinstance(what, Development) else None, "A map system has no constants")
     if measure is not None:
         raise ModelValueError("Of a map system cells and walls are counted, and nothing else is measured")
@@ -283,7 +323,7 @@ def _map_chart(what: MapSystem | Development, n: Any, measure: object, log: bool
     counts = [tuple(map(float, column)) for column in zip(*found.counts, strict=True)]
     kinds = (1, "walls"), (2, "cells")
     curves = tuple(Curve(tuple(enumerate(counts[place])), SERIES[place], label) for place, label in kinds)
-    return CurveChart(curves, Axis(column_label("step"), True), Axis("number", True, log))
+    return CurveChart(curves, Axis(column_label("step"), True), Axis("number", True, bool(log)))
 
 
 def _stage_shares(net: Stages, n: object) -> ShareChart:

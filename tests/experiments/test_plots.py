@@ -45,7 +45,7 @@ PLOTS: Mapping[str, Callable[[], Plot]] = {
     "extinction": lambda: ensemble(system("K8"), 300, "*", steps=9).plot(),
     "runs": lambda: ensemble(system("K8"), 60, "*", steps=range(10)).plot(),
     "phases": lambda: sweep(system("J4"), SPANS, "rate").plot(),
-    "meta-rule": lambda: plot({"with the meta-rule": derive(WALK, 20), "without it": derive(WALK, 20, short=0)}),
+    "meta-rule": lambda: plot({"with the meta-rule": derive(WALK, 20, short=1), "without it": derive(WALK, 20, short=0)}),
     "continuity": lambda: plot({f"a = {a}": timed(system("P7"), a=a) for a in ("2.1673", 2, "2.4")}, 3),
     "stages": lambda: plot(stages(system("P2")), 20),
     "frequencies": lambda: plot(growth(system("P3"))),

@@ -6,7 +6,7 @@ from abc import ABC, abstractmethod
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property, partial
-from math import ceil, floor, inf, isfinite, log10
+from math import ceil, floor, inf, isfinite, log10, nan
 from statistics import fmean, stdev
 from typing import TYPE_CHECKING, Any, NamedTuple, TypeAlias
 
@@ -45,6 +45,11 @@ class Axis(NamedTuple):
     label: str
     whole: bool = False
     log: bool = False
+
+    @property
+    def title(self) -> str:
+        """The label, with a word about a logarithmic scale."""
+        return f"{self.label} on a logarithmic scale" if self.log else self.label
 
 
 class Chart(ABC):
@@ -124,14 +129,14 @@ def set_paper(ax: Axes, across: Axis, up: Axis, size: float | None) -> None:
     ax.set_axisbelow(True)
     if size is None:
         ax.set_xlabel(across.label)
-        ax.set_ylabel(up.label)
+        ax.set_ylabel(up.title)
     else:
         for side in ("top", "right", "left"):
             ax.spines[side].set_visible(False)
         ax.spines["bottom"].set(color=theme().quiet, linewidth=1)
         ax.tick_params(length=0, labelsize=size - 1, labelcolor=theme().ink, pad=6)
         _write(ax, size, across.label, (0.5, 0), (0, -26), "center", "top", xycoords="axes fraction")
-        _write(ax, size, up.label, (0, 1), (0, 14), "left", "bottom", xycoords="axes fraction")
+        _write(ax, size, up.title, (0, 1), (0, 14), "left", "bottom", xycoords="axes fraction")
     for axis, one in ((ax.xaxis, across), (ax.yaxis, up)):
         axis.set_major_locator(MaxNLocator(MOST_TICKS, steps=[1, 2, 5, 10], integer=one.whole, min_n_ticks=1))
         axis.set_minor_locator(NullLocator())
@@ -201,8 +206,10 @@ def name_label(name: str) -> str:
 
 ABOVE, BELOW, LEFT = 44, 56, 62
 """The room around the axes, in pixels."""
-LABEL_DISTANCE = 18
-"""Between two labels at the ends of curves, in pixels."""
+LABEL_DISTANCE, LEADER = 18, 16
+"""Between two labels at the ends of curves, in pixels; how far a line leads to labels of which one has moved from its curve."""
+NEAR = 3
+"""Curves that are nowhere farther apart, in pixels, are one line to the eye."""
 MOST_DOTS = 40
 """A curve of more points has no dots on it."""
 DASHES = ("solid", (0, (6, 4)), (0, (2, 4)), (0, (10, 4)), (0, (8, 3, 2, 3)), (0, (3, 3)))
@@ -232,13 +239,36 @@ class CurveChart(Chart):
     @cached_property
     def text(self) -> str:
         (left, right), (_, most) = self._span(0), self._span(1)
-        named = [plain(curve.label) for curve in self.curves if curve.label]
+        named = [plain(curve.label) for curve in self._drawn if curve.label]
         names = f" ({', '.join(named)})" if named else ""
-        many = sum(not curve.dots for curve in self.curves)
+        many = sum(not curve.dots for curve in self._drawn)
         return (
-            f"{many} curve{'s' * (many != 1)}{names} of {plain(self.up.label)}, {plain(self.across.label)} from "
+            f"{many} curve{'s' * (many != 1)}{names} of {plain(self.up.title)}, {plain(self.across.label)} from "
             f"{tick_text(left)} to {tick_text(right)}, largest {tick_text(most)}"
         )
+
+    @cached_property
+    def _drawn(self) -> tuple[Curve, ...]:
+        """The curves, of which those that are one line to the eye are drawn once."""
+        groups: list[list[Curve]] = []
+        for curve in self.curves:
+            near = (group for group in groups if curve.label and group[0].label and self._one_line(group[0], curve))
+            found = next(near, None)
+            if found is None:
+                groups.append([curve])
+            else:
+                found.append(curve)
+        return tuple(group[0]._replace(label=_common_label(group)) for group in groups)
+
+    def _one_line(self, first: Curve, second: Curve) -> bool:
+        """Whether two curves cannot be told apart; on a logarithmic scale wherever both are seen, at most steps."""
+        if [x for x, _ in first.points] != [x for x, _ in second.points]:
+            return False
+        pairs = [(a, b) for (_, a), (_, b) in zip(first.points, second.points, strict=True)]
+        seen = [(log10(a), log10(b)) for a, b in pairs if a > 0 and b > 0] if self.up.log else pairs
+        low, high = map(log10, self._limits) if self.up.log else self._limits
+        near = NEAR * (high - low) / (HEIGHT - ABOVE - BELOW)
+        return first.points == second.points or (2 * len(seen) > len(pairs) and all(abs(a - b) <= near for a, b in seen))
 
     def _span(self, axis: int) -> tuple[float, float]:
         values = [point[axis] for curve in self.curves for point in curve.points]
@@ -246,17 +276,17 @@ class CurveChart(Chart):
 
     @property
     def margins(self) -> tuple[float, float, float, float]:
-        numbers = log_ticks(*self._log_limits, self.up.whole) if self.up.log else self._span(1)
+        numbers = log_ticks(*self._limits, self.up.whole) if self.up.log else self._span(1)
         left = max(LEFT, 16 + max((width(tick_text(number), SIZE - 1) for number in numbers), default=0))
-        return left, 24 + max((width(curve.label, SIZE) for curve in self.curves), default=0), ABOVE, BELOW
+        return left, 24 + LEADER * self._led + max((width(curve.label, SIZE) for curve in self._drawn), default=0), ABOVE, BELOW
 
     def paint(self, ax: Axes, size: float | None = SIZE) -> None:
         """Draw the curves, those of many first."""
         if self.up.log:
             ax.set_yscale("log")
         set_paper(ax, self.across, self.up, size)
-        loud = [curve for curve in self.curves if not (curve.quiet or curve.dots)]
-        for curve in self.curves:
+        loud = [curve for curve in self._drawn if not (curve.quiet or curve.dots)]
+        for curve in self._drawn:
             broken = curve in loud and not self.unbroken
             dashes = DASHES[loud.index(curve) % len(DASHES)] if broken else "none" if curve.dots else "solid"
             self._paint_curve(ax, curve, dashes)
@@ -264,51 +294,150 @@ class CurveChart(Chart):
         self._paint_labels(ax, size)
 
     def _paint_curve(self, ax: Axes, curve: Curve, dashes: object) -> None:
-        points = [point for point in curve.points if point[1] > 0] if self.up.log else [*curve.points]
-        xs, ys = [x for x, _ in points], [y for _, y in points]
+        xs, ys = [x for x, _ in curve.points], [nan if self.up.log and y <= 0 else y for _, y in curve.points]
         if curve.quiet:
             ax.plot(xs, ys, color=line(curve.colour), alpha=0.3, linewidth=1, clip_on=False)
             return
-        dots: Any = {"marker": "o" if len(points) <= MOST_DOTS else None, "markersize": 5, "markeredgewidth": 0}
+        dots: Any = {"marker": "o" if len(xs) <= MOST_DOTS else None, "markersize": 5, "markeredgewidth": 0}
         dots |= {"label": curve.label} if curve.label else {}
         ax.plot(xs, ys, color=line(curve.colour), linewidth=2, linestyle=dashes, clip_on=False, **dots)
 
     def _set_limits(self, ax: Axes) -> None:
         """From the first to the last point, and from 0 where that is near."""
-        (left, right), (least, most) = self._span(0), self._span(1)
+        left, right = self._span(0)
         ax.set_xlim((left, right) if left < right else (left - 0.5, left + 0.5))
+        ax.set_ylim(*self._limits)
         if self.up.log:
-            ax.set_ylim(*self._log_limits)
-            ax.set_yticks(log_ticks(*self._log_limits, self.up.whole))
-            return
-        bottom = 0.0 if 0 <= least <= most / 2 or least == most >= 0 else least - 0.05 * (most - least)
-        ax.set_ylim(bottom, most + 0.03 * (most - bottom) if most > bottom else bottom + 1)
+            ax.set_yticks(log_ticks(*self._limits, self.up.whole))
 
-    @property
-    def _log_limits(self) -> tuple[float, float]:
-        seen = [y for curve in self.curves for _, y in curve.points if y > 0] or [1.0]
-        return min(seen) / 1.2, 1.2 * max(seen)
+    @cached_property
+    def _limits(self) -> tuple[float, float]:
+        if self.up.log:
+            seen = [y for curve in self.curves for _, y in curve.points if y > 0] or [1.0]
+            return min(seen) / 1.2, 1.2 * max(seen)
+        least, most = self._span(1)
+        bottom = 0.0 if 0 <= least <= most / 2 or least == most >= 0 else least - 0.05 * (most - least)
+        return bottom, most + 0.03 * (most - bottom) if most > bottom else bottom + 1
 
     def _paint_labels(self, ax: Axes, size: float | None) -> None:
         """The names of curves at their ends; in somebody's figure in a legend within the axes."""
-        named = [curve for curve in self.curves if curve.label and curve.points]
+        named = [curve for curve in self._drawn if curve.label and curve.points]
         if size is None:
             if named:
                 ax.legend()
             return
-        room = HEIGHT - ABOVE - BELOW
-        to_axes = ax.transData + ax.transAxes.inverted()
-        ends = [float(to_axes.transform(curve.points[-1])[1]) * room for curve in named]
-        for curve, place in zip(named, spread(ends, LABEL_DISTANCE), strict=True):
-            ink = text_colour(curve.colour)
-            _write(ax, size, curve.label, (1, place / room), (10, 0), "left", "center", ink, xycoords="axes fraction")
+        room, across = HEIGHT - ABOVE - BELOW, ax.get_position().width * WIDTH
+        for curve, end, place in zip(named, *self._places, strict=True):
+            if self._led:
+                xs, ys = (1 + 6 / across, 1 + (6 + LEADER) / across), (end / room, place / room)
+                ax.plot(xs, ys, color=theme().quiet, linewidth=1, transform=ax.transAxes, clip_on=False)
+            at, away = (1, place / room), (10 + LEADER * self._led, 0)
+            _write(ax, size, curve.label, at, away, "left", "center", text_colour(curve.colour), xycoords="axes fraction")
+
+    @cached_property
+    def _places(self) -> tuple[list[float], list[float]]:
+        """How high the curves with names end above the axis, and where the names stand, in pixels."""
+        low, high = self._limits
+        lasts = [curve.points[-1][1] for curve in self._drawn if curve.label and curve.points]
+        heights = (
+            log10(max(last, low) / low) / log10(high / low) if self.up.log else (last - low) / (high - low) for last in lasts
+        )
+        ends = [height * (HEIGHT - ABOVE - BELOW) for height in heights]
+        return ends, spread(ends, LABEL_DISTANCE, 0)
+
+    @property
+    def _led(self) -> bool:
+        """Whether lines lead from the curves to their names, as some stand elsewhere."""
+        return any(abs(end - place) > LABEL_DISTANCE for end, place in zip(*self._places, strict=True))
 
 
-def spread(places: Sequence[float], distance: float) -> list[float]:
-    """Places moved apart as little as needed, so that no two are nearer than a distance.
+def _common_label(curves: Sequence[Curve]) -> str:
+    """The names of curves in one line: symbols as F = L, or F ≈ L if they differ a little, with the value that they always
+    have; others with commas."""
+    first, labels = curves[0], [curve.label for curve in curves]
+    values = {y for _, y in first.points}
+    if any("=" in label or "$" not in label for label in labels):
+        return ", ".join(labels)
+    same = all(curve.points == first.points for curve in curves)
+    signs = ["=" if curve.points == first.points else "≈" for curve in curves[1:]]
+    joined = " ".join((labels[0], *(f"{sign} {label}" for sign, label in sorted(zip(signs, labels[1:], strict=True)))))
+    return f"{joined} = {tick_text(*values)}" if same and len(values) == 1 else joined
 
-    >>> spread([0, 3, 50], 10)
-    [-3.5, 6.5, 50.0]
+
+ROW, BAR, LEAST_BAR = 44, 0.72, 4
+"""The height of a row of bars in pixels, and of its highest bar to that of the row; narrower bars stand without gaps."""
+
+
+@dataclass(frozen=True)
+class RowsChart(Chart):
+    """Small numbers at each step as bars, a row for each curve with a scale of its own; numbers over the bars where there is
+    room."""
+
+    curves: tuple[Curve, ...]
+    across: Axis
+    up: Axis
+
+    @cached_property
+    def text(self) -> str:
+        many = len(self.curves)
+        names = ", ".join(plain(curve.label) for curve in self.curves if curve.label)
+        xs, ys = zip(*(point for curve in self.curves for point in curve.points), strict=True)
+        return (
+            f"{many} row{'s' * (many != 1)} of bars{names and f' ({names})'} of {plain(self.up.label)}, "
+            f"{plain(self.across.label)} from {tick_text(min(xs))} to {tick_text(max(xs))}, largest {tick_text(max(ys))}"
+        )
+
+    @property
+    def height(self) -> int:
+        return ABOVE + BELOW + ROW * len(self.curves)
+
+    @property
+    def margins(self) -> tuple[float, float, float, float]:
+        left = max(LEFT, 16 + max(width(curve.label, SIZE) for curve in self.curves))
+        return left, 24 + max(width(_summary(curve), SIZE - 1) for curve in self.curves), ABOVE, BELOW
+
+    def paint(self, ax: Axes, size: float | None = SIZE) -> None:
+        """Draw the rows, the first on top; in somebody's figure the values of each stand beside its name."""
+        several = len({max(y for _, y in curve.points) for curve in self.curves}) > 1
+        words = f"{self.up.label}, each row on a scale of its own" if several and size is not None else self.up.label
+        set_paper(ax, self.across, self.up._replace(label=words), size)
+        first, last = (choose(x for curve in self.curves for x, _ in curve.points) for choose in (min, max))
+        left, right, _, _ = self.margins
+        room = (WIDTH - left - right) / (last - first + 1)
+        for row, curve in enumerate(self.curves):
+            self._paint_row(ax, size, curve, -row, room)
+        ax.set_xlim(first - 0.5, last + 0.5)
+        ax.set_ylim(1 - len(self.curves), 1)
+        names = [curve.label if size is not None else f"{curve.label} {_summary(curve)}".strip() for curve in self.curves]
+        ax.set_yticks([-row for row in range(len(names))], names, va="bottom")
+
+    def _paint_row(self, ax: Axes, size: float | None, curve: Curve, foot: float, room: float) -> None:
+        xs, ys = zip(*curve.points, strict=True)
+        written = size is not None and room >= 4 + max(width(tick_text(y), SIZE - 3) for y in ys)
+        unit = BAR * (0.75 if written else 1) / max(*ys, 1)
+        edges = [xs[0] - 0.5, *(x + 0.5 for x in xs)]
+        if room < LEAST_BAR:
+            ax.stairs([foot + unit * y for y in ys], edges, baseline=foot, fill=True, color=line(curve.colour), linewidth=0)
+        else:
+            ax.bar(xs, [unit * y for y in ys], 0.8, foot, color=line(curve.colour), linewidth=0, clip_on=False)
+        if size is None:
+            return
+        for x, y in curve.points if written else ():
+            _write(ax, size - 3, tick_text(y), (x, foot + unit * y), (0, 1), "center", "bottom")
+        _write(ax, size - 1, _summary(curve), (1, foot + 0.1), (10, 0), "left", "bottom", xycoords=("axes fraction", "data"))
+
+
+def _summary(curve: Curve) -> str:
+    """The value of a row that has one, else the range of its values."""
+    least, most = (choose(y for _, y in curve.points) for choose in (min, max))
+    return f"always {tick_text(most)}" if least == most else f"{tick_text(least)} to {tick_text(most)}"
+
+
+def spread(places: Sequence[float], distance: float, least: float = -inf) -> list[float]:
+    """Places moved apart as little as needed, so that no two are nearer than a distance, and none is less than the least.
+
+    >>> spread([0, 3, 50], 10), spread([0, 3, 50], 10, 0)
+    ([-3.5, 6.5, 50.0], [0, 10, 50.0])
     """
     groups: list[tuple[float, int]] = []
     for place in sorted(places):
@@ -317,6 +446,8 @@ def spread(places: Sequence[float], distance: float) -> list[float]:
             (first, some), (second, more) = groups[-2:]
             groups[-2:] = [((first * some + second * more) / (some + more), some + more)]
     found = [middle + distance * (number - (many - 1) / 2) for middle, many in groups for number in range(many)]
+    for number, place in enumerate(found):
+        found[number] = max(place, least if number == 0 else found[number - 1] + distance)
     order = sorted(range(len(places)), key=places.__getitem__)
     return [found[order.index(place)] for place in range(len(places))]
 

@@ -10,6 +10,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
+import numpy as np
 from matplotlib.backend_bases import GraphicsContextBase, RendererBase
 from matplotlib.colors import to_hex
 from matplotlib.path import Path as Outline
@@ -19,7 +20,6 @@ from lsys_kit.pictures.plots.lettering import spans, width
 from lsys_kit.pictures.shapes import Group, Look, Path, Shape, Text
 
 if TYPE_CHECKING:
-    import numpy as np
     from matplotlib.figure import Figure
     from matplotlib.font_manager import FontProperties
     from matplotlib.transforms import Transform
@@ -86,7 +86,8 @@ class ShapesRenderer(RendererBase):
     ) -> None:
         """Draw markers, all of which are dots: strokes without length and with round ends."""
         broad = marker_path.get_extents(marker_trans).width
-        places = ((trans + self._down).transform(path.vertices) + NUDGE).round().astype(int).tolist()
+        centres = (trans + self._down).transform(path.vertices)
+        places = (centres[np.isfinite(centres).all(axis=1)] + NUDGE).round().astype(int).tolist()
         if broad and rgbFace is not None:
             dots = "".join(f"M{x} {y}h0" for x, y in places)
             look = Look(stroke=to_hex(rgbFace), stroke_width=round(10 * broad), stroke_linecap="round")
