@@ -624,6 +624,7 @@ LEFT_OUT: Mapping[str, str] = {
         "Progress.state",
         "Progress.__repr__",
         "Verdict.__repr__",
+        "Verdict.described",
         "Verdict.with_more",
         "Mending.__repr__",
         "Practice.next",
