@@ -391,6 +391,16 @@ def test_nobody_is_shut_out(opened: Callable[..., Page], name: str, scheme: Any)
     assert page.evaluate("document.documentElement.scrollWidth <= innerWidth")
 
 
+def test_nothing_of_a_panel_lies_over_what_is_said_of_python(opened: Callable[..., Page]) -> None:
+    page = opened(LESSON, 400)
+    expect(page.locator("[data-part]:not([data-open])")).to_have_count(0)
+    under = """(tabs) => {
+        const bar = document.querySelector(".kit-bar"), { left, top, width } = bar.getBoundingClientRect();
+        scrollBy({ top: tabs.getBoundingClientRect().top - top, behavior: "instant" });
+        return [1, 3, 5, 7].every((part) => bar.contains(document.elementFromPoint(left + (width * part) / 8, top + 12))); }"""
+    assert page.locator(".lsys-tabs:visible").last.evaluate(under)
+
+
 # Links
 
 

@@ -68,7 +68,7 @@ export function askForEntries({ model, el }) {
 }
 
 // The first entry of a cell that is right now, if it was another one.
-const earlier = (mark, first, now) => (mark === "right" && first && first.trim() !== now.trim() ? worded("first you said {entry}", { entry: first }) : "");
+const earlier = (mark, first, now) => (mark === "right" && first && first.replace(/\s/g, "") !== now.replace(/\s/g, "") ? worded("first you said {entry}", { entry: first }) : "");
 
 function shown(box, mark, word = "", before = "") {
   mark.textContent = word ? [`${SIGNS[word]} ${worded(word)}`, before].filter(Boolean).join("; ") : "";
