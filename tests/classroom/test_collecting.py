@@ -255,6 +255,7 @@ def test_exercises_of_ones_own_are_known(forked, tmp_path, monkeypatch):
     assert rows[1]["1.1"] == "1.0"
 
 
+@pytest.mark.slow
 def test_where_exercises_are_not_known_it_is_said_what_to_name(tmp_path, capsys):
     (tmp_path / "in").mkdir()
     (tmp_path / "in" / "ann.ipynb").write_text(answered("a", "ferns.1"))

@@ -59,6 +59,7 @@ def data(text: str) -> Any:
     return json.loads(found[1])
 
 
+@pytest.mark.slow
 def test_python_of_the_network_is_named_with_the_hash_of_each_of_its_files(live: Answering) -> None:
     python = data(page(live))["python"]["python"]
     assert python == {"address": f"https://cdn.jsdelivr.net/npm/pyodide@{TOLD['version']}/", "files": TOLD["files"]}

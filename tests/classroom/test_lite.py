@@ -47,6 +47,7 @@ def test_the_stored_lock_file_is_that_of_the_pinned_pyodide(pytestconfig: pytest
     assert (pyodide_folder(pytestconfig) / LOCK).read_bytes() == STORED
 
 
+@pytest.mark.slow
 def test_pyodide_or_a_wheel_has_all_that_the_kit_needs_new_enough(lock: Any, made: tuple[Wheel, ...]) -> None:
     there = {name: each["version"] for name, each in lock["packages"].items()} | {each.name: each.version for each in made}
     needed = [each for each in map(Requirement, distribution(KIT).requires or ()) if each.marker is None]
@@ -63,6 +64,7 @@ def test_a_pyodide_whose_packages_are_too_old_is_refused(lock: Any) -> None:
         wheels({**lock, "packages": old})
 
 
+@pytest.mark.slow
 def test_a_wheel_is_whole_and_the_same_every_time(lock: Any, made: tuple[Wheel, ...]) -> None:
     assert [each.content for each in wheels(lock)] == [each.content for each in made]
     for each in made:

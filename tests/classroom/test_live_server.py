@@ -391,6 +391,7 @@ def test_heads_that_never_end_keep_nobody_waiting(fresh: Running) -> None:
         each.close()
 
 
+@pytest.mark.slow
 def test_several_classes_know_nothing_of_each_other(tmp_path: Path) -> None:
     with running(tmp_path, names=("10a", "10b")) as found:
         first, second = found.server.classes.values()
@@ -436,6 +437,7 @@ def test_panels_are_answered_as_a_kernel_answers(live: Running) -> None:
     assert wrong["mistake"]["line"] == 2
 
 
+@pytest.mark.slow
 def test_exercises_are_answered_and_the_class_hears_of_it(fresh: Running) -> None:
     assert ask(fresh, 41, kind="check", id="1.1", answer="al al br", sent=1)["said"] == "Almost"
     assert ask(fresh, 42, kind="check", id="1.1", answer="bl ar bl ar ar", sent=1)["said"] == "Correct"
@@ -447,6 +449,7 @@ def test_exercises_are_answered_and_the_class_hears_of_it(fresh: Running) -> Non
     assert (seen["solved"], seen["stuck"], seen["replies"][0]["count"]) == (1, 1, 1)
 
 
+@pytest.mark.slow
 def test_a_phone_sends_no_more_plants_than_the_wall_has_room_for(fresh: Running) -> None:
     fresh.room.session.planted[f"{52:032x}"] = MOST_OF_A_PHONE
     assert "plants already" in ask(fresh, 52, kind="plant", text="axiom: F", sent=1)["mistake"]["message"]
@@ -470,6 +473,7 @@ def test_exercises_without_end_follow_what_was_right(live: Running) -> None:
         assert "mistake" in ask(live, 56 + len(str(odd)), kind="practice", **{**wanted, **odd})
 
 
+@pytest.mark.slow
 def test_plants_come_to_the_wall_and_are_taken_away(fresh: Running) -> None:
     assert "description" in ask(fresh, 51, kind="plant", text="axiom: F\nF -> F[+F]F\nsteps: 3", sent=1)
     assert "mistake" in ask(fresh, 51, kind="plant", text="axiom: <script>", sent=2)
